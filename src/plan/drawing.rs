@@ -23,6 +23,7 @@ const FAINT: u8 = 180;
 const FAINTEST: u8 = 225;
 
 /// The pixels of a plan image by lightness, wall and colour.
+#[derive(Clone)]
 pub(super) struct Drawing {
     pub(super) width: usize,
     pub(super) height: usize,

@@ -9,6 +9,7 @@ use super::layer::{self, Layer};
 use super::paint::Painted;
 use super::scale::{PlanScale, ScaleSource};
 use super::tones::USUAL_THRESHOLD;
+use super::understand::Understood;
 use super::vector::{self, Layers, Vector};
 use super::{
     Drawn, FloorPlan, PlanClass, PlanError, PlanOptions, Pose, box_doors, corrections, crop, doors, doubts, guess,
@@ -248,12 +249,11 @@ fn find_floor(
     let seeds: Vec<_> = options.floor.iter().map(|p| p.to_m(&plan)).collect();
     let white = is_corrected.then(|| plan.floor.clone());
     let is_drawing = understood.is_some();
-    let outside = understood.as_ref().map(|understood| &understood.outside[..]);
     let mut lack = None;
     if may_lack {
-        lack = choose_if_possible(&mut plan, options.narrowest_m, &seeds, outside);
+        lack = choose_if_possible(&mut plan, options.narrowest_m, &seeds, understood.as_ref());
     } else {
-        regions::choose(&mut plan, options.narrowest_m, &seeds, outside)?;
+        regions::choose(&mut plan, options.narrowest_m, &seeds, understood.as_ref())?;
     }
     match understood {
         Some(understood) => {
@@ -287,13 +287,13 @@ fn choose_if_possible(
     plan: &mut FloorPlan,
     narrowest_m: f64,
     seeds: &[crate::math::Vec2],
-    outside: Option<&[u8]>,
+    understood: Option<&Understood>,
 ) -> Option<PlanError> {
     let white = plan.floor.clone();
-    let mut lack = regions::choose(plan, narrowest_m, seeds, outside).err()?;
+    let mut lack = regions::choose(plan, narrowest_m, seeds, understood).err()?;
     if matches!(lack, PlanError::SeedNotFloor { .. }) {
         plan.floor.clone_from(&white);
-        match regions::choose(plan, narrowest_m, &[], outside) {
+        match regions::choose(plan, narrowest_m, &[], understood) {
             Ok(()) => return Some(lack),
             Err(other) => lack = other,
         }

@@ -3,7 +3,8 @@
 use super::clearance::{dilate, erode};
 use super::components::{Components, Neighbours};
 use super::spaces::{Spaces, split};
-use super::{FloorPlan, NARROWEST_OPENING_M, PlanError, Region, RegionRole, depths};
+use super::understand::Understood;
+use super::{FloorPlan, NARROWEST_OPENING_M, PlanClass, PlanError, Region, RegionRole, depths};
 use crate::math::Vec2;
 
 /// Share of its area that other spaces need for a space with an image corner to be outside.
@@ -27,14 +28,14 @@ const LEAST_LISTED_M2: f64 = 0.1;
 ///
 /// Spaces are found for a person of `narrowest_m`. Floor are the spaces with a point of `seeds`. Without seeds, floor
 /// are the spaces that are not outside and have at least two openings, or if there are none, the largest; and others
-/// with a door to the paper around.
+/// with a door to the paper around, or with stairs, as upper floors on the same sheet have them.
 ///
-/// `outside` marks the paper around the building, where it is known already.
+/// Where the drawing is understood, the paper around the building is known already.
 pub(super) fn choose(
     plan: &mut FloorPlan,
     narrowest_m: f64,
     seeds: &[Vec2],
-    outside: Option<&[u8]>,
+    understood: Option<&Understood>,
 ) -> Result<(), PlanError> {
     let width = plan.width_px as usize;
     let in_px = |metres: f64| metres / plan.metres_per_pixel;
@@ -51,8 +52,8 @@ pub(super) fn choose(
     }
     let mut paper = None;
     // With the width of the widest door, where that has told the paper.
-    let cut: Option<(Vec<u8>, f64)> = match outside {
-        Some(outside) => Some((outside.iter().zip(&white).map(|(&o, &w)| o & w).collect(), 0.0)),
+    let cut: Option<(Vec<u8>, f64)> = match understood {
+        Some(Understood { outside, .. }) => Some((outside.iter().zip(&white).map(|(&o, &w)| o & w).collect(), 0.0)),
         None => {
             let find = |door_m: f64, share: f64, goes_on: bool| {
                 let door_px = in_px(door_m);
@@ -76,6 +77,12 @@ pub(super) fn choose(
             if !plan.scanned && seeds.is_empty() {
                 let least_px = LEAST_BUILDING_M2 / (plan.metres_per_pixel * plan.metres_per_pixel);
                 is_entered = entered(&white, &spaces, &cut, width, door_px);
+                let classes = understood.map_or(&[][..], |understood| &understood.classes);
+                for (&number, _) in spaces.label.iter().zip(classes).filter(|(_, class)| **class == PlanClass::Stairs) {
+                    if number > 0 {
+                        is_entered[usize::from(number) - 1] = true;
+                    }
+                }
                 is_entered.iter_mut().zip(&spaces.all).for_each(|(is, space)| *is &= space.area as f64 >= least_px);
             }
             paper = Some(cut);

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::divide::NONE;
-use super::grid::{BLOCKED, Grid, OUTSIDE, WALL};
+use super::grid::{BLOCKED, Grid, OUTSIDE, STAIRS, WALL};
 use crate::math::{Rect, Vec2, vec2};
 use crate::plan::FloorPlan;
 
@@ -64,7 +64,41 @@ pub(super) fn find(plan: &FloorPlan, grid: &Grid, room: &[u16]) -> Vec<Entrance>
     for (number, (at_m, width_m, room, _)) in doors.into_iter().enumerate() {
         entrances.push(Entrance { name: format!("door {}", number + 1), opening: None, at_m, width_m, room });
     }
+    let from_stairs = stairs(grid, room, &entrances);
+    for (number, (at_m, width_m, room)) in from_stairs.into_iter().enumerate() {
+        entrances.push(Entrance { name: format!("stairs {}", number + 1), opening: None, at_m, width_m, room });
+    }
     entrances
+}
+
+/// Stairs of floors without another way in, as upper floors are: the middle of each, its width, and its room.
+fn stairs(grid: &Grid, room: &[u16], entrances: &[Entrance]) -> Vec<(Vec2, f64, usize)> {
+    let mut found = Vec::new();
+    for floor in grid.groups(|cell| room[cell] != NONE, |cell| grid.beside(cell)) {
+        let is_within = |entrance: &Entrance| floor.iter().any(|&cell| usize::from(room[cell]) == entrance.room);
+        if entrances.iter().any(is_within) {
+            continue;
+        }
+        let within: std::collections::BTreeSet<usize> = floor.into_iter().collect();
+        for flight in grid.groups(|cell| within.contains(&cell) && grid.has(cell, STAIRS), |cell| grid.beside(cell)) {
+            let area = bounds(grid, &flight);
+            let (middle, width_m) = (area.min.lerp(area.max, 0.5), area.width().min(area.height()) + grid.cell_m);
+            let nearest = flight.iter().min_by(|&&a, &&b| {
+                grid.centre(a).distance(middle).total_cmp(&grid.centre(b).distance(middle)).then(a.cmp(&b))
+            });
+            found.extend(nearest.map(|&cell| (grid.centre(cell), width_m, usize::from(room[cell]))));
+        }
+    }
+    found
+}
+
+/// The rectangle around the middles of cells.
+fn bounds(grid: &Grid, cells: &[usize]) -> Rect {
+    let first = grid.centre(cells[0]);
+    cells.iter().map(|&cell| grid.centre(cell)).fold(Rect::around(first, first), |all, p| Rect {
+        min: vec2(all.min.x.min(p.x), all.min.y.min(p.y)),
+        max: vec2(all.max.x.max(p.x), all.max.y.max(p.y)),
+    })
 }
 
 /// Gaps through which floor meets the outside: middle, width, room and first cell.
@@ -81,12 +115,7 @@ fn doors(grid: &Grid, room: &[u16]) -> Vec<(Vec2, f64, usize, usize)> {
     let mut doors = Vec::new();
     for members in grid.groups(is_edge, around) {
         let first = members[0];
-        let mut bounds = Rect::around(grid.centre(first), grid.centre(first));
-        for &cell in &members {
-            let p = grid.centre(cell);
-            bounds.min = vec2(bounds.min.x.min(p.x), bounds.min.y.min(p.y));
-            bounds.max = vec2(bounds.max.x.max(p.x), bounds.max.y.max(p.y));
-        }
+        let bounds = bounds(grid, &members);
         let width_m = bounds.min.distance(bounds.max) + grid.cell_m;
         if !(DOOR_M[0]..=DOOR_M[1]).contains(&width_m) {
             continue;

@@ -9,6 +9,7 @@ mod cropped;
 mod floors;
 mod fronts;
 mod furnished;
+mod glass;
 mod halls;
 mod levels;
 mod lobby;

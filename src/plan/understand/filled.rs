@@ -6,8 +6,8 @@ use super::net::Net;
 
 /// Share of a building that is enclosed and joined by doors, from which no other walls are tried, and by which others have to
 /// do better.
-const WELL_CLOSED: f64 = 0.85;
-const BETTER: f64 = 0.05;
+pub(super) const WELL_CLOSED: f64 = 0.85;
+pub(super) const BETTER: f64 = 0.05;
 
 /// Finds the net of walls that are drawn as outlines or by hatches, or as both.
 ///

@@ -1,5 +1,6 @@
 //! Grids on an image, turned so that walls of one direction run along their rows.
 
+use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -37,6 +38,17 @@ impl Frame {
         Frame { image, size: [(u1 - u).ceil() as usize, (v1 - v).ceil() as usize], corner, along, across }
     }
 
+    /// A grid on the image whose rows run at an angle, radians from 0 to half a turn; upright if that is about upright.
+    pub(super) fn towards(image: [usize; 2], angle: f64) -> Frame {
+        const UPRIGHT: f64 = 0.01;
+        let quarters = angle / FRAC_PI_2;
+        match quarters.round() {
+            nearest if (quarters - nearest).abs() * FRAC_PI_2 > UPRIGHT => Frame::turned(image, angle),
+            1.0 => Frame::upright(image).transposed(),
+            _ => Frame::upright(image),
+        }
+    }
+
     /// The same with rows and columns exchanged.
     pub(super) fn transposed(self) -> Frame {
         Frame { size: [self.size[1], self.size[0]], along: self.across, across: self.along, ..self }
@@ -48,6 +60,12 @@ impl Frame {
 
     pub(super) fn place(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| self.corner[k] + u * self.along[k] + v * self.across[k])
+    }
+
+    /// The place in the grid of one in the image.
+    pub(super) fn within(&self, at: [f64; 2]) -> [f64; 2] {
+        let off = [0, 1].map(|k| at[k] - self.corner[k]);
+        [self.along, self.across].map(|way| off[0] * way[0] + off[1] * way[1])
     }
 
     pub(super) fn pixel(&self, at: [f64; 2]) -> Option<usize> {

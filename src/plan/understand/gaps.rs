@@ -37,6 +37,13 @@ pub(super) struct Gap {
 }
 
 impl Gap {
+    /// A window with panes of glass, from place to place along and across its frame.
+    pub(super) fn pane(frame: Frame, [from, to]: [f64; 2], [first, end]: [f64; 2]) -> Gap {
+        let [from, to, first, end] = [from, to, first, end].map(|place| place.round().max(0.0) as usize);
+        let rows = vec![[from, to]; end.saturating_sub(first).max(1)];
+        Gap { frame, first, rows, strokes: 2, slides: false, turns: false, at_end: false, ends: [0; 2] }
+    }
+
     /// From where to where the gap's middle row goes, and where the middle of the wall is, in the gap's frame.
     pub(super) fn middle(&self) -> ([f64; 2], f64) {
         let across = self.first as f64 + self.rows.len() as f64 * 0.5;
@@ -140,18 +147,27 @@ pub(super) fn mask<'g>(gaps: impl IntoIterator<Item = &'g Gap>, pixels: usize) -
 }
 
 /// What gaps may be, pixels.
-pub(super) struct Limits {
+pub(super) struct Limits<'a> {
     pub(super) shortest: usize,
+    /// The same of windows.
+    pub(super) shortest_pane: usize,
     pub(super) longest: usize,
     pub(super) thinnest: usize,
     pub(super) thickest: usize,
+    /// Directions in which gaps are sought besides those of walls.
+    pub(super) slanted: &'a [f64],
 }
 
 /// Finds the gaps of a wall mask, in walls of all directions; strokes are counted in `ink`, both non-zero.
 pub(super) fn find(wall: &[u8], ink: &[u8], width: usize, limits: &Limits) -> Vec<Gap> {
     let image = [width, wall.len() / width];
     let outline = trace(wall, width);
-    let slanted = directions::slanted(&outline, limits.shortest, limits.thinnest);
+    let mut slanted = directions::slanted(&outline, limits.shortest, limits.thinnest);
+    for &angle in limits.slanted {
+        if !slanted.iter().any(|&other| directions::is_same(angle, other)) {
+            slanted.push(angle);
+        }
+    }
     let turned = |angle| Frame::turned(image, angle);
     let frames: Vec<Frame> = match directions::skew(&outline, image) {
         Some(skew) => {
@@ -323,6 +339,14 @@ fn along_rows(wall: &[u8], ink: &[u8], limits: &Limits, frame: Frame) -> Vec<Gap
         let has_ends = [false, true].into_iter().all(|forwards| is_end(wall, width, gap, forwards, BOTH_ENDS));
         gap.slides = has_ends && slides(ink, width, gap);
     }
+    // Lights beside a door or a window, behind a narrow pier.
+    let (short, mut found): (Vec<Gap>, Vec<Gap>) = found.into_iter().partition(|gap| gap.length() < limits.shortest);
+    let is_light = |gap: &Gap| {
+        gap.strokes >= 2
+            && found.iter().any(|other| overlaps(&gap.widened(limits.shortest), other) && !overlaps(gap, other))
+    };
+    let lights: Vec<Gap> = short.into_iter().filter(is_light).collect();
+    found.extend(lights);
     found
 }
 
@@ -390,7 +414,7 @@ fn gaps_of(row: &[u8], limits: &Limits) -> Vec<[usize; 2]> {
     let mut last_wall = None;
     for x in places(row) {
         if let Some(last) = last_wall
-            && (limits.shortest..=limits.longest).contains(&(x - last - 1))
+            && (limits.shortest_pane..=limits.longest).contains(&(x - last - 1))
         {
             gaps.push([last + 1, x]);
         }

@@ -28,9 +28,13 @@ const LOPSIDED: f64 = 0.09;
 const FEWEST_TEETH: usize = 6;
 /// Larger side of such a field, metres; halves of crossed wardrobes are larger.
 const LARGEST_TOOTH_M: f64 = 0.45;
-/// Larger side of a field between two slanted lines of a hatch, metres, and share of its box that it fills at most.
+/// Larger side of a field between two slanted lines of a hatch, metres, that of one which ends along the faces of an upright wall,
+/// and share of its box that it fills at most.
 const LARGEST_SLANTED_M: f64 = 0.75;
+const LARGEST_SHEARED_M: f64 = 1.3;
 const SLANTED_FILL: f64 = 0.72;
+/// Most stripes beside each other where a wall runs along its hatch, from either end.
+const STRIPES: usize = 3;
 /// How far it leans at least: correlation of the x and y of its pixels. Rectangles have none.
 const LEANS: f64 = 0.25;
 /// Greatest thickness of a hatch's lines, metres; outlines are thicker.
@@ -143,8 +147,9 @@ pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> 
     let fields = Components::of(&white, width, 1, Neighbours::Four);
     let is_slanted = |field: &&Component| {
         let [w, h] = field.size().map(f64::from);
-        let may_be = w.min(h) >= 2.0 && w.max(h) * metres_per_pixel <= LARGEST_SLANTED_M;
-        may_be && field.area as f64 <= SLANTED_FILL * w * h && leans(&fields, field)
+        let size = w.max(h) * metres_per_pixel;
+        let may_be = w.min(h) >= 2.0 && size <= LARGEST_SHEARED_M && field.area as f64 <= SLANTED_FILL * w * h;
+        may_be && leans(&fields, field) && (size <= LARGEST_SLANTED_M || is_sheared(&fields, field))
     };
     let mut slanted = vec![0u8; dark.len()];
     for field in fields.all.iter().filter(is_slanted) {
@@ -187,15 +192,24 @@ pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> 
     if !slanted.contains(&1) {
         return solid;
     }
-    // What is left at the ends of walls, in their corners, and where they run along the hatch, behind its thin lines.
-    let beside = grow(&slanted, width, ((THIN_M / metres_per_pixel).round() as usize).max(1));
+    // What is left at the ends of walls, in their corners, and where they run along the hatch, behind its thin lines: one stripe
+    // beside the other.
+    let thin = ((THIN_M / metres_per_pixel).round() as usize).max(2);
     let rests = Components::of(&inverted(&solid), width, 1, Neighbours::Four);
-    let mut filled = solid.clone();
-    for rest in rests.all.iter().filter(|rest| rests.touches(rest, &beside, width)) {
+    let is_rest = |rest: &&Component| {
         let is_small = f64::from(rest.larger_side()) * metres_per_pixel <= LARGEST_TOOTH_M;
         let is_thin = || thickness(&solid, width, &rests, rest) * metres_per_pixel <= THICKEST_BAR_M;
-        if is_small || leans(&rests, rest) && is_thin() {
+        is_small || leans(&rests, rest) && is_thin()
+    };
+    let mut left: Vec<&Component> = rests.all.iter().filter(is_rest).collect();
+    let (mut filled, mut last) = (solid.clone(), slanted);
+    for _ in 0..STRIPES {
+        let beside = grow(&last, width, thin);
+        let next: Vec<&Component> = left.extract_if(.., |rest| rests.touches(rest, &beside, width)).collect();
+        last.fill(0);
+        for rest in next {
             rests.paint(rest, &mut filled, width, 1);
+            rests.paint(rest, &mut last, width, 1);
         }
     }
     filled
@@ -281,6 +295,21 @@ fn leans(fields: &Components, field: &Component) -> bool {
     let count = field.area as f64;
     let spread = |k: usize| squares[k] * count - sum[k] * sum[k];
     (product * count - sum[0] * sum[1]).abs() >= LEANS * (spread(0) * spread(1)).sqrt()
+}
+
+/// Whether a field is as wide in all its rows, or as high in all its columns, as between the faces of a wall; treads of slanted
+/// stairs have corners.
+fn is_sheared(fields: &Components, field: &Component) -> bool {
+    const EVEN: f64 = 0.88;
+    let [w, h] = field.size();
+    let mut columns = vec![0; w as usize];
+    let mut widest = 0;
+    for run in fields.runs(field) {
+        widest = widest.max(run.to - run.from);
+        columns[(run.from - field.min[0]) as usize..(run.to - field.min[0]) as usize].iter_mut().for_each(|n| *n += 1);
+    }
+    let most = columns.into_iter().max().unwrap_or(0);
+    [widest * h, most * w].into_iter().any(|all| field.area as f64 >= EVEN * f64::from(all))
 }
 
 /// Fills long narrow fields between two lines. Fields in pairs beside each other are windows and stay.
@@ -403,4 +432,51 @@ fn outline(dark: &[u8], width: usize, fields: &Components, field: &Component) ->
         }
     }
     edges
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lines of one pixel at 45 degrees, so many pixels apart along the rows, within what `is_wall` tells, with a border.
+    fn hatched(apart: i32, is_wall: impl Fn(i32, i32) -> bool) -> (Vec<u8>, Vec<u8>) {
+        const SIZE: i32 = 200;
+        let places = || (0..SIZE * SIZE).map(|at| (at % SIZE, at / SIZE));
+        let wall: Vec<u8> = places().map(|(x, y)| u8::from(is_wall(x, y))).collect();
+        let is_line = |(x, y): (i32, i32)| {
+            let is_border = [(-1, 0), (1, 0), (0, -1), (0, 1)].iter().any(|(dx, dy)| !is_wall(x + dx, y + dy));
+            is_wall(x, y) && (is_border || (x + y) % apart == 0)
+        };
+        (places().map(|place| u8::from(is_line(place))).collect(), wall)
+    }
+
+    fn filled_share(dark: &[u8], wall: &[u8]) -> f64 {
+        let filled = fill_hatches(dark, 200, 1.0 / 28.0);
+        let count = |mask: &[u8]| mask.iter().filter(|&&on| on != 0).count() as f64;
+        let both: Vec<u8> = filled.iter().zip(wall).map(|(&filled, &wall)| filled & wall).collect();
+        count(&both) / count(wall)
+    }
+
+    /// Walls of 0.7 m whose lines are 20 cm apart were left as lines, and so were stripes where a wall runs along its hatch.
+    #[test]
+    fn wide_hatches_of_thick_walls_are_filled() {
+        let (dark, wall) = hatched(8, |x, y| (20..180).contains(&x) && (50..70).contains(&y));
+        assert!(filled_share(&dark, &wall) > 0.97, "{} of a wall", filled_share(&dark, &wall));
+        // Upright, then about along the hatch.
+        let bent = |x: i32, y: i32| {
+            (20..40).contains(&x) && (100..180).contains(&y)
+                || (20..100).contains(&x) && y < 101 && (0..26).contains(&(y - 87 + (x - 20) * 9 / 10))
+        };
+        let (dark, wall) = hatched(8, bent);
+        assert!(filled_share(&dark, &wall) > 0.95, "{} of a bent wall", filled_share(&dark, &wall));
+    }
+
+    /// Treads of slanted stairs have corners.
+    #[test]
+    fn slanted_stairs_are_no_hatch() {
+        // Eight treads of 28 cm by 1.2 m.
+        let tread = |x: i32, y: i32| (0..88).contains(&(x + y - 143)) && (-24..24).contains(&(y - x));
+        let (dark, wall) = hatched(11, tread);
+        assert!(filled_share(&dark, &wall) < 0.4, "{} of the stairs", filled_share(&dark, &wall));
+    }
 }

@@ -9,19 +9,21 @@ mod doubtful;
 mod filled;
 mod frame;
 mod gaps;
+mod glazing;
 mod hollow;
 mod leaves;
+mod lettering;
 mod lines;
 mod net;
 mod partitions;
 mod pieces;
 mod rooms;
-mod tags;
 
 use std::cell::Cell;
 
 use self::gaps::Gap;
-use self::net::{Colours, Net, Sought, WIDEST_DOOR_M, WIDEST_ENTRANCE_M};
+use self::glazing::Glazing;
+use self::net::{Hints, Net, Sought, WIDEST_DOOR_M, WIDEST_ENTRANCE_M};
 use self::pieces::{Evidence, LARGEST_LETTER_M};
 use self::rooms::Rooms;
 use super::components::{Component, Components, Neighbours};
@@ -187,7 +189,7 @@ fn understand_all(drawing: &Drawing, metres_per_pixel: f64) -> Option<Understood
             *class = PlanClass::Wall;
         }
     }
-    if !is_connected(&classes, &inside, width) {
+    if !net::is_connected(&classes, &inside, width) {
         return None;
     }
     let is_outside = |at: usize| u8::from(inside[at] == 0 && !classes[at].is_solid() && classes[at] != PlanClass::Door);
@@ -232,8 +234,9 @@ fn ink_and_net(drawing: &Drawing, metres_per_pixel: f64) -> Option<(Vec<u8>, Net
     let faint = thick::strokes(&drawing.faint_strokes(), drawing.width, STROKE_M / metres_per_pixel);
     let mut all_ink = ink.clone();
     all_ink.iter_mut().zip(faint).for_each(|(ink, faint)| *ink |= faint);
-    tags::drop([&mut ink, &mut all_ink], drawing.width, metres_per_pixel);
-    let net = find_net(drawing, [&ink, &all_ink], Colours { panes: &panes, bars: &bars }, metres_per_pixel)?;
+    lettering::drop_tags([&mut ink, &mut all_ink], drawing.width, metres_per_pixel);
+    let net =
+        find_net(drawing, [&ink, &all_ink], Hints { panes: &panes, bars: &bars, slanted: &[] }, metres_per_pixel)?;
     Some((all_ink, net))
 }
 
@@ -294,17 +297,51 @@ pub(super) fn leaf_lengths(drawing: &Drawing, metres_per_pixel: f64) -> Vec<f64>
     lengths.map(|length| length * factor as f64).collect()
 }
 
-/// Finds the walls: a building whose rooms nothing joins only if there is no other.
+/// Finds the walls, and glass fronts where a building is open without them.
 ///
 /// The second of `inks` has fainter strokes too, as partitions between thick walls may be.
-fn find_net(drawing: &Drawing, inks: [&[u8]; 2], colours: Colours, metres_per_pixel: f64) -> Option<Net> {
+fn find_net(drawing: &Drawing, inks: [&[u8]; 2], hints: Hints, metres_per_pixel: f64) -> Option<Net> {
+    let width = drawing.width;
+    let glazing = Glazing::of(inks[0], width, metres_per_pixel);
+    let hints = Hints { slanted: &glazing.slanted(), ..hints };
+    let closed = |net: &Option<Net>| net.as_ref().map_or(0.0, |net| net.enclosed * net.joined(width));
+    let plain = find_walls(drawing, inks, hints, metres_per_pixel);
+    if closed(&plain) >= filled::WELL_CLOSED {
+        return plain;
+    }
+    let fronts = glazing.fronts();
+    if fronts.is_empty() {
+        return plain;
+    }
+    // They reach into the walls at their ends, or into each other.
+    let mut glazed = drawing.clone();
+    let [mut ink, mut all_ink] = inks.map(<[u8]>::to_vec);
+    for at in fronts.iter().flat_map(|front| front.widened(front.thickness() as usize).pixels()) {
+        glazed.lightness[at] = 0;
+        [&mut glazed.dark, &mut ink, &mut all_ink].into_iter().for_each(|mask| mask[at] = 1);
+    }
+    let mut found = find_walls(&glazed, [&ink, &all_ink], hints, metres_per_pixel);
+    if closed(&found) <= closed(&plain) + filled::BETTER {
+        return plain;
+    }
+    if let Some(net) = &mut found {
+        let is_of_building = |front: &Gap| front.pixels().iter().any(|&at| net.wall[at] != 0);
+        let fronts: Vec<Gap> = fronts.into_iter().filter(is_of_building).collect();
+        fronts.iter().flat_map(Gap::pixels).for_each(|at| net.wall[at] = 0);
+        net.windows.extend(fronts);
+    }
+    found
+}
+
+/// Finds the walls: a building whose rooms nothing joins only if there is no other.
+fn find_walls(drawing: &Drawing, inks: [&[u8]; 2], hints: Hints, metres_per_pixel: f64) -> Option<Net> {
     let was_sealed = Cell::new(false);
     let is_open = |net: &Net| {
         let is_sealed = net.doors.is_empty() && net.joined(drawing.width) < CONNECTED;
         was_sealed.set(was_sealed.get() || is_sealed);
         !is_sealed
     };
-    let sought = |is_it: &dyn Fn(&Net) -> bool| net_of_walls(drawing, inks, colours, metres_per_pixel, is_it);
+    let sought = |is_it: &dyn Fn(&Net) -> bool| net_of_walls(drawing, inks, hints, metres_per_pixel, is_it);
     sought(&is_open).or_else(|| was_sealed.get().then(|| sought(&|_| true)).flatten())
 }
 
@@ -313,12 +350,12 @@ fn find_net(drawing: &Drawing, inks: [&[u8]; 2], colours: Colours, metres_per_pi
 fn net_of_walls(
     drawing: &Drawing,
     [ink, all_ink]: [&[u8]; 2],
-    colours: Colours,
+    hints: Hints,
     metres_per_pixel: f64,
     is_it: &dyn Fn(&Net) -> bool,
 ) -> Option<Net> {
     let (dark, width) = (&drawing.dark, drawing.width);
-    let mut strokes = without_lettering(ink, width, metres_per_pixel);
+    let mut strokes = lettering::without(ink, width, metres_per_pixel);
     // The two lines of a frame are no hollow wall.
     border::drop(&mut strokes, ink, width, metres_per_pixel);
     border::drop_fine(&mut strokes, ink, width, metres_per_pixel);
@@ -335,7 +372,7 @@ fn net_of_walls(
         is_massive: false,
         stroke_px: 0,
         is_framed: true,
-        colours,
+        hints,
     };
     let net_in = |ink: &[u8], core: &[u8], filled: &[u8], sought: &Sought| {
         let net = Net::find(core, filled, dark, ink, width, metres_per_pixel, sought)?;
@@ -377,11 +414,11 @@ fn net_of_walls(
     let filled = || {
         let of = |strokes: &[u8]| filled::net([strokes, &core], width, metres_per_pixel, drawing.clean, find);
         let of_all = of(&strokes)?;
-        if !colours.bars.contains(&1) {
+        if !hints.bars.contains(&1) {
             return Some(of_all);
         }
         // Furniture and doors of another colour than walls are no walls, however they are outlined.
-        let of_plain = of(&without(colours.bars)).filter(|net| closed(net) >= AS_CLOSED * closed(&of_all));
+        let of_plain = of(&without(hints.bars)).filter(|net| closed(net) >= AS_CLOSED * closed(&of_all));
         Some(of_plain.unwrap_or(of_all))
     };
     if let Some(net) = find(&core, dark, 0).map(with_hall) {
@@ -396,7 +433,7 @@ fn net_of_walls(
         let net = of_filled.unwrap_or(net);
         let search =
             |core: &[u8], thickest: usize| net_in(all_ink, core, core, &Sought { is_framed: false, ..usual(thickest) });
-        let strokes = if all_ink == ink { strokes } else { without_lettering(all_ink, width, metres_per_pixel) };
+        let strokes = if all_ink == ink { strokes } else { lettering::without(all_ink, width, metres_per_pixel) };
         return Some(partitions::added(net, &strokes, all_ink, width, metres_per_pixel, search));
     }
     if let Some(net) = filled() {
@@ -441,34 +478,6 @@ fn lies_between(mask: &[u8], width: usize, at: usize, reach: usize) -> bool {
     let is_near =
         |beside: fn(usize, usize) -> usize, step: usize| (1..=reach).any(|k| is_on(mask, beside(at, k * step)));
     [1, width].into_iter().any(|step| is_near(usize::wrapping_sub, step) && is_near(usize::wrapping_add, step))
-}
-
-/// Strokes without groups of letters.
-fn without_lettering(ink: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
-    let pieces = Components::of(ink, width, 1, Neighbours::Eight);
-    let small = |p: &&Component| {
-        let [w, h] = p.size().map(f64::from);
-        let is_block = p.area as f64 >= 0.8 * w * h && w.min(h) * metres_per_pixel >= 0.12;
-        w.max(h) * metres_per_pixel <= LARGEST_LETTER_M && !is_block
-    };
-    let letters: Vec<&Component> = pieces.all.iter().filter(small).collect();
-    let mut strokes = ink.to_vec();
-    for letter in groups(&letters).into_iter().filter(|group| group.len() >= FEWEST_STROKES).flatten() {
-        pieces.paint(letter, &mut strokes, width, 0);
-    }
-    strokes
-}
-
-/// Whether people reach most of the floor inside; if not, doors were not understood.
-fn is_connected(classes: &[PlanClass], inside: &[u8], width: usize) -> bool {
-    let free =
-        |(class, &inside): (&PlanClass, &u8)| u8::from(*class == PlanClass::Door || (inside != 0 && !class.is_solid()));
-    let free: Vec<u8> = classes.iter().zip(inside).map(free).collect();
-    let is_built = |(class, &inside): (&PlanClass, &u8)| {
-        u8::from(inside != 0 || matches!(class, PlanClass::Wall | PlanClass::Window | PlanClass::Door))
-    };
-    let built: Vec<u8> = classes.iter().zip(inside).map(is_built).collect();
-    net::joined(&free, &built, width) >= CONNECTED
 }
 
 /// Names strokes that are neither wall nor furniture: door symbols, lettering, frames, lines.

@@ -1,5 +1,6 @@
 //! The net of walls in a drawing: thick strokes, and hollow or hatched ones once filled.
 
+use super::super::PlanClass;
 use super::super::components::{Component, Components, Neighbours, Run};
 use super::super::doors::bend;
 use super::super::drawing::is_on;
@@ -77,13 +78,15 @@ pub(super) struct Net {
     pub(super) enclosed: f64,
 }
 
-/// What is drawn in colour, 1 each; empty without any.
+/// What a drawing shows beside its walls. What is drawn in colour is 1 each; empty without any.
 #[derive(Clone, Copy)]
-pub(super) struct Colours<'a> {
+pub(super) struct Hints<'a> {
     /// Strokes in the blue of panes.
     pub(super) panes: &'a [u8],
-    /// Strokes in other colours.
+    /// Strokes in other hints.
     pub(super) bars: &'a [u8],
+    /// Directions of slanted windows, radians below a right angle.
+    pub(super) slanted: &'a [f64],
 }
 
 /// What walls and doors are sought.
@@ -98,7 +101,7 @@ pub(super) struct Sought<'a> {
     pub(super) stroke_px: usize,
     /// Whether a sheet's frame may be around them.
     pub(super) is_framed: bool,
-    pub(super) colours: Colours<'a>,
+    pub(super) hints: Hints<'a>,
 }
 
 impl Net {
@@ -112,7 +115,7 @@ impl Net {
         ink: &[u8],
         width: usize,
         metres_per_pixel: f64,
-        &Sought { thickest, widest_m, is_massive, stroke_px, is_framed, colours }: &Sought,
+        &Sought { thickest, widest_m, is_massive, stroke_px, is_framed, hints }: &Sought,
     ) -> Option<Net> {
         // Fills join the strokes of frames that stand apart.
         let mut core = core.to_vec();
@@ -125,8 +128,14 @@ impl Net {
         let mut wall = open(&core, width, side);
         drop(core);
         drop_crumbs(&mut wall, width, (thinnest * 0.8).max(LEAST_COLUMN_M / metres_per_pixel).max(LEAST_COLUMN_PX));
-        let limits =
-            Limits { shortest: px(0.5), longest: px(16.0), thinnest: ((thinnest * 0.75) as usize).max(2), thickest };
+        let limits = Limits {
+            shortest: px(0.5),
+            shortest_pane: px(0.15).max(2),
+            longest: px(16.0),
+            thinnest: ((thinnest * 0.75) as usize).max(2),
+            thickest,
+            slanted: hints.slanted,
+        };
         let is_wide = |gap: &Gap| (px(ENTRANCE_M[0])..=px(ENTRANCE_M[1])).contains(&gap.length());
         let is_entrance = |gap: &Gap| gap.turns || gap.slides && is_wide(gap);
         if usual >= MUCH_THICKER * thinnest {
@@ -144,7 +153,7 @@ impl Net {
         // A door may be closed by lines along both faces of the wall; its leaf tells it from a window.
         let has_leaf = |gap: &Gap| {
             let hung = || leaves::hung(gap, &strokes, metres_per_pixel);
-            gap.length() <= px(WIDEST_DOOR_M) && !hung().is_empty() || gap.turns
+            (limits.shortest..=px(WIDEST_DOOR_M)).contains(&gap.length()) && !hung().is_empty() || gap.turns
         };
         let share = |gap: &Gap, mask: &[u8]| {
             let pixels = gap.pixels();
@@ -152,10 +161,10 @@ impl Net {
             on as f64 / pixels.len().max(1) as f64
         };
         // A bar of colour is a single line, however thick.
-        found.iter_mut().filter(|gap| share(gap, colours.bars) >= BAR_SHARE).for_each(|gap| gap.strokes = 1);
+        found.iter_mut().filter(|gap| share(gap, hints.bars) >= BAR_SHARE).for_each(|gap| gap.strokes = 1);
         let is_window = |gap: &Gap| {
             (gap.strokes >= 2
-                || gap.strokes == 1 && share(gap, colours.panes) >= PANE_SHARE
+                || gap.strokes == 1 && share(gap, hints.panes) >= PANE_SHARE
                 || gap.strokes == 1 && gap.length() > px(WIDEST_CLOSED_DOOR_M) && gap.length() <= px(WIDEST_PANE_M))
                 && !is_entrance(gap)
                 && !has_leaf(gap)
@@ -228,7 +237,7 @@ impl Net {
         if only_gates && !doors.iter().any(|gap| gap.leads_out(&inside)) {
             doors.extend(windows.extract_if(.., |gap| is_gate(gap)));
         }
-        let may_open = |gap: &Gap| is_single(gap) && share(gap, colours.panes) < PANE_SHARE;
+        let may_open = |gap: &Gap| is_single(gap) && share(gap, hints.panes) < PANE_SHARE;
         doubtful::open_closed_rooms(
             &mut doors,
             &mut windows,
@@ -285,6 +294,18 @@ pub(super) fn joined(free: &[u8], built: &[u8], width: usize) -> f64 {
     let all = areas.iter().map(|[all, _]| all).sum::<usize>() as f64;
     let large = areas.iter().filter(|[of_building, _]| *of_building as f64 >= LEAST * all);
     if all > 0.0 { large.map(|[_, largest]| largest).sum::<usize>() as f64 / all } else { 1.0 }
+}
+
+/// Whether people reach most of the floor inside; if not, doors were not understood.
+pub(super) fn is_connected(classes: &[PlanClass], inside: &[u8], width: usize) -> bool {
+    let free =
+        |(class, &inside): (&PlanClass, &u8)| u8::from(*class == PlanClass::Door || (inside != 0 && !class.is_solid()));
+    let free: Vec<u8> = classes.iter().zip(inside).map(free).collect();
+    let is_built = |(class, &inside): (&PlanClass, &u8)| {
+        u8::from(inside != 0 || matches!(class, PlanClass::Wall | PlanClass::Window | PlanClass::Door))
+    };
+    let built: Vec<u8> = classes.iter().zip(inside).map(is_built).collect();
+    joined(&free, &built, width) >= super::CONNECTED
 }
 
 /// What is drawn beside walls.

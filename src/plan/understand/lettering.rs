@@ -1,7 +1,8 @@
-//! Tags of doors, windows and rooms: outlines of one size with letters in them. They lie on paper, not on the floor.
+//! Lettering, and tags of doors, windows and rooms: outlines of one size with letters in them. They lie on paper, not on the floor.
 
 use super::super::components::{Component, Components, Neighbours};
-use super::pieces::{are_in_line, encloses};
+use super::super::symbols::{FEWEST_STROKES, groups};
+use super::pieces::{LARGEST_LETTER_M, are_in_line, encloses};
 
 /// Greatest sides of a tag, metres, and its least length, in its height: seats with numbers are not so slender.
 const TALLEST_M: f64 = 0.55;
@@ -18,7 +19,7 @@ const FEWEST: usize = 4;
 const ALIKE_PX: u32 = 2;
 
 /// Takes tags, with what is written in them, off the second ink as far as they are in the first.
-pub(super) fn drop(inks: [&mut [u8]; 2], width: usize, metres_per_pixel: f64) {
+pub(super) fn drop_tags(inks: [&mut [u8]; 2], width: usize, metres_per_pixel: f64) {
     let [ink, others] = inks;
     let pieces = Components::of(ink, width, 1, Neighbours::Eight);
     let metres = |px: u32| f64::from(px) * metres_per_pixel;
@@ -79,4 +80,20 @@ fn are_written(pieces: &Components, tag: &Component, letters: &[&Component]) -> 
         && letters.len() > 1
         && letters.iter().any(|letter| !encloses(pieces, letter))
         && are_in_line(letters, tall)
+}
+
+/// Strokes without groups of letters.
+pub(super) fn without(ink: &[u8], width: usize, metres_per_pixel: f64) -> Vec<u8> {
+    let pieces = Components::of(ink, width, 1, Neighbours::Eight);
+    let small = |p: &&Component| {
+        let [w, h] = p.size().map(f64::from);
+        let is_block = p.area as f64 >= 0.8 * w * h && w.min(h) * metres_per_pixel >= 0.12;
+        w.max(h) * metres_per_pixel <= LARGEST_LETTER_M && !is_block
+    };
+    let letters: Vec<&Component> = pieces.all.iter().filter(small).collect();
+    let mut strokes = ink.to_vec();
+    for letter in groups(&letters).into_iter().filter(|group| group.len() >= FEWEST_STROKES).flatten() {
+        pieces.paint(letter, &mut strokes, width, 0);
+    }
+    strokes
 }
