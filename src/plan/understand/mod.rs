@@ -23,7 +23,7 @@ use std::cell::Cell;
 
 use self::gaps::Gap;
 use self::glazing::Glazing;
-use self::net::{Hints, Net, Sought, WIDEST_DOOR_M, WIDEST_ENTRANCE_M};
+use self::net::{CONNECTED, Hints, Net, Sought, WIDEST_DOOR_M, WIDEST_ENTRANCE_M};
 use self::pieces::{Evidence, LARGEST_LETTER_M};
 use self::rooms::Rooms;
 use super::components::{Component, Components, Neighbours};
@@ -51,8 +51,6 @@ const RING_PX: usize = 2;
 const MANY_WAYS_OUT: usize = 4;
 const FEWER_WAYS_OUT: usize = 2;
 const HALL_SHARE: f64 = 1.15;
-/// Least share of a building's floor that its doors connect.
-const CONNECTED: f64 = 0.6;
 /// Greatest thickness of walls with doors, metres; of those of churches and castles.
 const THICKEST_WALL_M: f64 = 0.9;
 const MASSIVE_WALL_M: f64 = 2.5;

@@ -14,6 +14,8 @@ use crate::math::sin_cos;
 
 /// Least share of the least box around a building that is enclosed by its walls.
 const ENCLOSED_SHARE: f64 = 0.45;
+/// Least share of a building's floor that its doors connect.
+pub(super) const CONNECTED: f64 = 0.6;
 /// Greatest width of a door, metres; of an opening to the outside, without which the walls enclose no building.
 pub(super) const WIDEST_DOOR_M: f64 = 2.6;
 pub(super) const WIDEST_ENTRANCE_M: f64 = 6.5;
@@ -305,7 +307,7 @@ pub(super) fn is_connected(classes: &[PlanClass], inside: &[u8], width: usize) -
         u8::from(inside != 0 || matches!(class, PlanClass::Wall | PlanClass::Window | PlanClass::Door))
     };
     let built: Vec<u8> = classes.iter().zip(inside).map(is_built).collect();
-    joined(&free, &built, width) >= super::CONNECTED
+    joined(&free, &built, width) >= CONNECTED
 }
 
 /// What is drawn beside walls.
