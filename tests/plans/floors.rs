@@ -336,6 +336,8 @@ fn two_floors_on_one_sheet_have_doors_windows_and_stairs() {
     let plan = canvas.read(Some(1.0 / 30.0));
     assert_eq!([plan.doors.len(), plan.windows.len()], [7, 6]);
     let stairs = plan.classes.iter().filter(|&&class| class == PlanClass::Stairs).count() as f64 / 900.0;
-    // Nobody reaches those of the upper floor.
-    assert!((0.8 * 5.04..1.15 * 5.04).contains(&stairs), "{stairs} m2 of stairs");
+    // People come to the upper floor by its stairs.
+    assert!((0.8 * 10.08..1.15 * 10.08).contains(&stairs), "{stairs} m2 of stairs");
+    let above = canvas.floor_in(&plan, [[24.5, 5.5], [43.0, 6.8]]);
+    assert!(above > 0.99, "{above} of the upper hall is floor");
 }

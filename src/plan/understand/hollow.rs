@@ -194,7 +194,8 @@ pub(super) fn fill_hatches(dark: &[u8], width: usize, metres_per_pixel: f64) -> 
     }
     // What is left at the ends of walls, in their corners, and where they run along the hatch, behind its thin lines: one stripe
     // beside the other.
-    let thin = ((THIN_M / metres_per_pixel).round() as usize).max(2);
+    // Where a pixel is wider than a line, soft edges make the line two pixels wide.
+    let thin = if metres_per_pixel > THIN_M { 2 } else { (THIN_M / metres_per_pixel).round() as usize };
     let rests = Components::of(&inverted(&solid), width, 1, Neighbours::Four);
     let is_rest = |rest: &&Component| {
         let is_small = f64::from(rest.larger_side()) * metres_per_pixel <= LARGEST_TOOTH_M;
